@@ -27,8 +27,8 @@ pub fn run(args: &VerifyArgs, cell: &Cell) -> Result<Option<u8>, Failure> {
     refuse_other_options(args)?;
     let fail = |message: String, hint: &str| Failure::Input(source.diagnostic(message).help(hint).into());
     if cell.has_steps() {
-        let message = "the proof is about steps, but `cplan verify` judges only proofs about arms with a goal";
-        return Err(fail(message.into(), "`cplan cell` has checked the proof of each step"));
+        let message = "the arms of the cell have steps, but `cplan verify` judges only proofs about arms without steps";
+        return Err(fail(message.into(), "`cplan cell` plans the cell again, with the same answer"));
     }
     let proof = Proof::deserialize(answer["proof"].take());
     let proof = proof.map_err(|error| {

@@ -84,18 +84,18 @@ fn lines(cell: &Cell, steps: Option<ProgramSteps>, counts: [usize; 2]) -> Option
     let [one, two] = [0, 1].map(|arm| {
         let Legs { legs, steps } = &both[arm].legs;
         let stage = |(step, part): &(usize, StepPart)| {
-            let Some(step) = steps.get(*step) else { return 0 };
+            let step = steps.get(*step)?;
             match part {
-                StepPart::Raising => step.raises.unwrap_or(step.moves),
-                StepPart::Motion => step.moves,
-                StepPart::Acts => step.acts.unwrap_or(step.moves),
+                StepPart::Raising => step.raises,
+                StepPart::Motion => Some(step.moves),
+                StepPart::Acts => step.acts,
             }
         };
-        let last = legs.last().map_or(0, |leg| leg.stage);
-        let of_line = parts[arm].iter().map(stage).chain([last]).collect();
-        Lines { stages: both[arm].stages.clone(), of_line }
+        let last = legs.last().map(|leg| leg.stage);
+        let of_line = parts[arm].iter().map(stage).chain([last]).collect::<Option<_>>()?;
+        Some(Lines { stages: both[arm].stages.clone(), of_line })
     });
-    let lines = [one, two];
+    let lines = [one?, two?];
     let precedences = Sequence::precedences(both.each_ref(), planned.each_ref().map(|own| &own.task));
     let handovers = precedences.iter().map(|precedence| {
         let (giver, taker) = (precedence.giver, 1 - precedence.giver);

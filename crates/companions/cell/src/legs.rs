@@ -2,7 +2,7 @@
 //! legs. A motion without steps is a single leg.
 
 use crate::curve::Curve;
-use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes, TurnTimes};
+use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes, turn_span};
 use crate::stage::StageTime;
 use cplan_geometry::Pose;
 use cplan_handling::{RecordedTurn, RecordedWrist};
@@ -217,7 +217,7 @@ impl Legs {
             let acting = step.acts.map(|stage| schedule.time(StageTime::Begin(stage)));
             let end = step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage)));
             let rest = [acting.unwrap_or(arrival), end];
-            let turning = step.turn.map(|turn| TurnTimes::of(turn, rest, step.released.is_some()));
+            let turn_span = step.turn.map(|turn| turn_span(turn, rest, step.released.is_some()));
             let begin = schedule.time(StageTime::Begin(step.moves));
             StepTimes {
                 number: number + 1,
@@ -232,7 +232,7 @@ impl Legs {
                 end,
                 released: step.released,
                 turn: step.turn,
-                turning,
+                turn_span,
                 lowered: step.lowered,
                 wrist: step.wrist.map(|wrist| RecordedWrist { begin: begin + wrist.begin, ..wrist }),
             }

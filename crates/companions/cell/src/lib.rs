@@ -69,4 +69,4 @@ pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
 pub use proof::{BoxProof, Contact, ContactBox, GoalContact, LinkPart, Proof, ProofError};
 pub use recorded::{BetweenFinding, NearPlace, judge_between};
 pub use recorded_steps::{JudgedSteps, ToolTimes, judge_steps};
-pub use schedule::{HandoverTimes, StepTimes, TurnTimes};
+pub use schedule::{HandoverTimes, StepTimes};

@@ -204,11 +204,13 @@ impl Search<'_> {
         let mut funnels = Funnels::new(self.coordinator.between(), self.coordinator.skew, ends, BOUND_BOXES);
         let pairs = points[0].iter().flat_map(|one| points[1].iter().map(move |two| [*one, *two]));
         let proven = funnels.proven(starts, pairs);
-        if proven > self.bound {
-            self.bound = proven * (1.0 - BOUND_ROUNDING);
-        }
         let boxes = BOUND_BOXES - funnels.budget;
-        self.tried.push(format!("no motions of both arms end by {:.3} s: proven with {boxes} boxes", self.bound));
+        self.tried.push(if proven > self.bound {
+            self.bound = proven * (1.0 - BOUND_ROUNDING);
+            format!("no motions of both arms end by {:.3} s: proven with {boxes} boxes", self.bound)
+        } else {
+            format!("a greater bound than {:.3} s: not proven with {boxes} boxes", self.bound)
+        });
     }
 
     /// Searches paths of both arms at once, in four joints.

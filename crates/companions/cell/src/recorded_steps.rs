@@ -7,7 +7,7 @@ use crate::Cell;
 use crate::assignment::assigned_tasks;
 use crate::curve::Curve;
 use crate::recorded::{BetweenFinding, judged_between, with_rests};
-use crate::schedule::{HandoverTimes, StepTimes, TurnTimes};
+use crate::schedule::{HandoverTimes, StepTimes, turn_span};
 use crate::sequence::handed_over;
 use crate::stage::{Stage, StagePairs};
 use crate::step_stages::{StageBuilder, StepScene};
@@ -18,15 +18,9 @@ use cplan_legs::Event;
 use cplan_model::Scene;
 use cplan_model::space::Path;
 use cplan_motion::MIN_INTERVAL;
-use cplan_recordings::{Judgement, MotionFindings, ReplayedStep, replay, verify_task};
+use cplan_recordings::{Judgement, MotionFindings, PLACE_TOLERANCE, ReplayedStep, TIME_TOLERANCE, replay, verify_task};
 use cplan_robot::InputError;
 use cplan_world::{LoadedRecording, Overrides};
-
-/// Largest amount by which a stated time may be wrong, seconds. It exceeds the rounding of clocks.
-const TIME_TOLERANCE: f64 = 1e-6;
-
-/// Largest difference between two places of one object, metres or radians, as for the places of one arm.
-const PLACE_TOLERANCE: f64 = 1e-6;
 
 /// Difference of two times, seconds, below which they are one sample.
 const SAME_TIME: f64 = 1e-9;
@@ -264,7 +258,7 @@ impl TimeLine {
                 end: last_end,
                 released,
                 turn: step.recorded.turn,
-                turning: step.recorded.turn.map(|turn| TurnTimes::of(turn, [acting, last_end], released.is_some())),
+                turn_span: step.recorded.turn.map(|turn| turn_span(turn, [acting, last_end], released.is_some())),
                 lowered: step.recorded.lowered,
                 wrist: step.recorded.wrist,
             });

@@ -72,31 +72,18 @@ pub struct StepTimes {
     pub released: Option<Pose>,
     /// The turn of the wrist with the object.
     pub turn: Option<RecordedTurn>,
-    /// The times of this turn.
-    pub turning: Option<TurnTimes>,
+    /// The beginning and the end of this turn.
+    pub turn_span: Option<[f64; 2]>,
     /// Values of the stroke's joint while the tool is lowered, before and after the motion, metres. `None` if it is raised.
     pub lowered: [Option<f64>; 2],
     /// The turn of the wrist to the value of its joint that the step states.
     pub wrist: Option<RecordedWrist>,
 }
 
-/// A turn of a carried object about the tip, while the arm rests.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TurnTimes {
-    /// Its beginning on the common clock, seconds.
-    pub begin: f64,
-    /// Its end on the common clock, seconds.
-    pub end: f64,
-    /// The angle by which it turns the object, radians.
-    pub angle: f64,
-}
-
-impl TurnTimes {
-    /// Returns the times of a turn at one end of a rest: at its beginning before a release, and at its end after a grasp.
-    pub(crate) fn of(turn: RecordedTurn, rest: [f64; 2], is_before_release: bool) -> Self {
-        let begin = if is_before_release { rest[0] } else { rest[1] - turn.seconds };
-        Self { begin, end: begin + turn.seconds, angle: turn.to - turn.from }
-    }
+/// Returns the beginning and the end of a turn at one end of a rest: at its beginning before a release, and at its end after a
+/// grasp.
+pub(crate) fn turn_span(turn: RecordedTurn, [begin, end]: [f64; 2], is_before_release: bool) -> [f64; 2] {
+    if is_before_release { [begin, begin + turn.seconds] } else { [end - turn.seconds, end] }
 }
 
 impl Scheduled {

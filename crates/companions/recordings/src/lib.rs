@@ -28,7 +28,7 @@ pub use findings::{
 };
 pub use plan_distance::{FarthestPlace, farthest_from_plan};
 pub use replay::{
-    Fault, GripperEvent, MisplacedJoint, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool,
-    misplaced_joints, replay,
+    Fault, GripperEvent, MisplacedJoint, OrderDeviation, PLACE_TOLERANCE, Replay, ReplayedStep, ReplayedTurn, StepTool,
+    TIME_TOLERANCE, misplaced_joints, replay,
 };
 pub use verify::{verify, verify_task};

@@ -3,7 +3,7 @@
 use super::Answer;
 use super::motions::ShownMotions;
 use super::page::short;
-use crate::{StepTimes, TurnTimes};
+use crate::StepTimes;
 use cplan_geometry::{Convex, Pose};
 use cplan_handling::{Holding, Object, Task};
 use cplan_model::{Grip, Scene};
@@ -34,8 +34,8 @@ struct Change {
 
 /// The place of an object between two changes.
 enum Place {
-    /// The arm carries the object, and its wrist turns it at some times.
-    Carried(Grip, Vec<TurnTimes>),
+    /// The arm carries the object, and its wrist turns it: beginning and end, seconds, and angle, radians, of each turn.
+    Carried(Grip, Vec<[f64; 3]>),
     /// The object lies there.
     Lies(Pose),
 }
@@ -126,7 +126,7 @@ impl Change {
                     Grip::Level { angle, point } => json!({ "level": rounded([angle, point.x, point.y]) }),
                 };
                 if !turns.is_empty() {
-                    change["turns"] = turns.iter().map(|turn| rounded([turn.begin, turn.end, turn.angle])).collect();
+                    change["turns"] = turns.iter().copied().map(rounded).collect();
                 }
             }
         }
@@ -146,7 +146,7 @@ fn changes(object: &Object, motions: &ShownMotions, scenes: [&Scene; 2]) -> Vec<
     for (time, arm, step) in events {
         let place = if let Some(released) = step.released {
             if let Some(Change { place: Place::Carried(_, turns), .. }) = changes.last_mut() {
-                turns.extend(step.turning);
+                turns.extend(turn(step));
             }
             pose = released;
             Place::Lies(released)
@@ -158,11 +158,16 @@ fn changes(object: &Object, motions: &ShownMotions, scenes: [&Scene; 2]) -> Vec<
                     Grip::Level { angle: pose.rotation.angle(), point: pose.inverse_point(model.tip_at(q)) }
                 }
             };
-            Place::Carried(grip, step.turning.into_iter().collect())
+            Place::Carried(grip, turn(step).into_iter().collect())
         };
         changes.push(Change { time, arm, place });
     }
     changes
+}
+
+/// Returns the beginning, the end and the angle of the turn in a step.
+fn turn(step: &StepTimes) -> Option<[f64; 3]> {
+    step.turn.zip(step.turn_span).map(|(turn, [begin, end])| [begin, end, turn.to - turn.from])
 }
 
 /// Returns the coordinates and the angle of a pose for the page.

@@ -34,11 +34,11 @@ use std::ops::RangeInclusive;
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
 /// inverse kinematics, and below the repeatability of any arm.
-pub(super) const PLACE_TOLERANCE: f64 = 1e-6;
+pub const PLACE_TOLERANCE: f64 = 1e-6;
 
 /// Largest amount by which a time may be too short, in seconds. It exceeds the rounding of clocks, and rests that are
 /// too short to be sampled. It is far below the precision of grippers.
-const TIME_TOLERANCE: f64 = 1e-6;
+pub const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A turn of the wrist that was checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
